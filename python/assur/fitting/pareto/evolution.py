@@ -13,15 +13,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur.fitting.pareto.archive import Archive
+from assur.fitting.pareto.archive import Archive, far_apart
+from assur.fitting.pareto.objectives import undominated
 
 if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.fitting.effort import Report
     from assur.fitting.pareto.candidates import Candidates, Scores
 
-# Random designs of the first generation, over the population: where few designs move, or keep the
-# conditions, a population of them alone would have nothing to begin with.
+# Random designs of which the first generation is chosen, over the population: where few designs
+# move, or keep the conditions, a population of them alone would have nothing to begin with.
 FIRST = 10
 
 
@@ -78,10 +79,7 @@ class Evolution:
             if asked is None or not len(asked):
                 # Every design that crossing gives is there already.
                 break
-            places = asked.get("X")
-            scores = self.candidates.measure(places)
-            kept = scores.misses <= 0.0
-            self.archive.add(places[kept], scores.costs[kept])
+            scores = self._measure(asked.get("X"))
             self.generation += 1
             _tell(evolve, asked, scores)
             part = budget.part(self.generation, self.candidates.evaluations)
@@ -89,11 +87,26 @@ class Evolution:
             report(min(part, 1.0), float(between))
 
     def _first(self) -> Float:
-        """Return random places, and that of the drawing."""
+        """Return the best of random places, and of the drawing."""
         shape = (FIRST * self.population, self.candidates.size)
         places = np.random.default_rng(self.seed).random(shape)
         drawn = self.candidates.drawn()
-        return places if drawn is None else np.concatenate([drawn, places])
+        if drawn is not None:
+            places = np.concatenate([drawn, places])
+        scores = self._measure(places)
+        keep_all = np.flatnonzero(scores.misses <= 0.0)
+        best = keep_all[undominated(scores.costs[keep_all])]
+        best = best[far_apart(scores.costs[best], self.population)]
+        nearest = np.argsort(scores.misses, kind="stable")
+        chosen = list(dict.fromkeys([*best.tolist(), *nearest.tolist()]))
+        return places[chosen[: self.population]]
+
+    def _measure(self, places: Float) -> Scores:
+        """Measure designs and keep those that keep all conditions."""
+        scores = self.candidates.measure(places)
+        kept = scores.misses <= 0.0
+        self.archive.add(places[kept], scores.costs[kept])
+        return scores
 
 
 def _nsga2(first: Float, population: int, candidates: Candidates, seed: int) -> Any:

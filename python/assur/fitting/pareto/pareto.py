@@ -40,8 +40,8 @@ if TYPE_CHECKING:
 
 __all__ = ["pareto"]
 
-# Fewer have nothing to cross; a generation of more takes minutes to rank.
-POPULATION = (4, 10_000)
+# Fewer have nothing to cross; pymoo compares each design with each, in time and memory.
+POPULATION = (4, 2_000)
 
 
 def pareto(
@@ -91,10 +91,10 @@ def pareto(
     where : iterable of Condition
         Conditions on metrics, as for `assur.sweep`: ``metric.min_transmission_angle("C") > 0.7``.
     population : int
-        Designs of a generation, 4 to 10 000, and the most that the front has in the end. With more
+        Designs of a generation, 4 to 2 000, and the most that the front has in the end. With more
         of them it has smaller gaps.
     generations : int
-        How many. The first has ten times the population, at random.
+        How many. The first is chosen among ten times the population, at random.
     evaluations : int, optional
         In place of generations: about how many designs to measure.
     time_limit : float, optional
