@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,14 +11,14 @@ from assur._arrays import short
 from assur._callers import level_of_caller
 from assur._validate import checked_threads, whole_number
 from assur.dynamics.machine import Machine
-from assur.errors import AssurWarning, FitError, InputError
+from assur.errors import AssurWarning, InputError
 from assur.fitting.effort import MOST_EVALUATIONS, checked_effort, reporter
-from assur.fitting.fit import drawn_size
-from assur.fitting.pareto.candidates import Candidates, unit_of
+from assur.fitting.pareto.candidates import Candidates
+from assur.fitting.pareto.conflict import no_design
 from assur.fitting.pareto.evolution import Budget, Evolution
 from assur.fitting.pareto.front import ParetoFront
 from assur.fitting.pareto.objectives import checked_objectives, undominated
-from assur.fitting.variables import checked_variables, matching_names
+from assur.fitting.pareto.space import bounded_variables
 from assur.fitting.wanted import MOST_SEED
 from assur.kinematics.mechanism import Mechanism
 from assur.kinematics.solve_arguments import q_or_deg
@@ -29,13 +28,12 @@ from assur.sweeps.measuring import Measuring
 from assur.sweeps.progress import silent
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     import numpy.typing as npt
 
     from assur.fitting.effort import Progress
     from assur.fitting.pareto.objectives import Objective
-    from assur.fitting.variables import Variables
     from assur.sweeps.terms import Condition, Metric
 
 __all__ = ["pareto"]
@@ -161,7 +159,7 @@ def pareto(
         message = f"mechanism is a batch of designs {m.shape}: one design is needed"
         raise InputError(message)
     objectives = checked_objectives(minimize, maximize)
-    variables = _bounded(m, vary, bounds, ties)
+    variables = bounded_variables(m, vary, bounds, ties)
     budget = _budget(generations, evaluations, time_limit)
     size = whole_number(population, "population", *POPULATION)
     sown = whole_number(seed, "seed", 0, MOST_SEED)
@@ -187,24 +185,6 @@ def pareto(
     return _measured(evolution, objectives, budget)
 
 
-def _bounded(m: Mechanism, vary: Any, bounds: Any, ties: Any) -> Variables:
-    """Return the variables, each within bounds of its own."""
-    if not isinstance(bounds, Mapping) or not bounds:
-        message = (
-            f"bounds is {short(bounds)}: a mapping of names to (least, greatest) is needed, "
-            "{'*.length': (0.1, 0.5)}: a population is spread over them"
-        )
-        raise InputError(message)
-    known = list(m.dimensions)
-    bounded = matching_names(known, bounds, "bounds", "*")
-    variables = checked_variables(m, bounded if vary is None else vary, bounds, ties, drawn_size(m))
-    for moves, _ in variables.each:
-        if (name := known[moves[0][0]]) not in bounded:
-            message = f"bounds: {name!r} varies and has none: give them, or leave it out of vary"
-            raise InputError(message)
-    return variables
-
-
 def _budget(generations: Any, evaluations: Any, time_limit: Any) -> Budget:
     count = whole_number(generations, "generations", 1, MOST_EVALUATIONS)
     if time_limit is not None:
@@ -219,10 +199,10 @@ def _measured(evolution: Evolution, objectives: list[Objective], budget: Budget)
     candidates = evolution.candidates
     places = evolution.archive.front()
     if not len(places):
-        raise _no_design(candidates, budget)
+        raise no_design(candidates, budget)
     measures = candidates.measuring.run(candidates.designs(places), silent)
     if not len(measures.kept):
-        raise _no_design(candidates, budget)
+        raise no_design(candidates, budget)
     costs = [goal.cost(measures[goal.name][measures.kept]) for goal in objectives]
     order = measures.kept[undominated(np.column_stack(costs))]
     return ParetoFront(
@@ -234,23 +214,3 @@ def _measured(evolution: Evolution, objectives: list[Objective], budget: Budget)
         evaluations=candidates.evaluations,
         elapsed=budget.elapsed,
     )
-
-
-def _no_design(candidates: Candidates, budget: Budget) -> FitError:
-    """Return the error that says what is in the way."""
-    tried = f"{candidates.evaluations} designs were measured in {budget.elapsed:.3g} s"
-    if not candidates.moving:
-        message = f"no design within the bounds moves over all of q and has all metrics: {tried}"
-        hint = "widen the bounds, vary more dimensions, or take fewer coordinates q"
-        return FitError(f"{message}; {hint}", hint=hint)
-    missed = [
-        f"{condition!r} by {miss * unit_of(condition):.3g}"
-        for condition, miss in zip(candidates.conditions, candidates.nearest, strict=True)
-        if miss > 0.0
-    ]
-    message = (
-        f"no design keeps all conditions: {tried}, {candidates.moving} of them move over all of q; "
-        f"the nearest misses {', '.join(missed)}"
-    )
-    hint = "relax what is missed, widen the bounds, or go on for more generations"
-    return FitError(f"{message}; {hint}", hint=hint)
