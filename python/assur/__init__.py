@@ -85,6 +85,8 @@ if TYPE_CHECKING:
     from assur.fitting.fits import Fits
     from assur.fitting.found import Fit
     from assur.fitting.linkage import LinkageFit
+    from assur.fitting.pareto.front import ParetoFront
+    from assur.fitting.pareto.pareto import pareto
     from assur.fitting.search import search
     from assur.kinematics.curve.design_defects import Defect
     from assur.kinematics.loci.maps import DesignMap
@@ -132,6 +134,7 @@ __all__ = [
     "Mechanism",
     "Motion",
     "MotionError",
+    "ParetoFront",
     "PositionError",
     "Pressure",
     "Remedy",
@@ -165,6 +168,7 @@ __all__ = [
     "laws",
     "load",
     "metric",
+    "pareto",
     "pictures",
     "rpm",
     "search",
@@ -215,6 +219,8 @@ _LATER = {
     "assur.fitting.fits": ("Fits",),
     "assur.fitting.found": ("Fit",),
     "assur.fitting.linkage": ("LinkageFit",),
+    "assur.fitting.pareto.front": ("ParetoFront",),
+    "assur.fitting.pareto.pareto": ("pareto",),
     "assur.fitting.search": ("search",),
     "assur.kinematics.curve.design_defects": ("Defect",),
     "assur.kinematics.loci.maps": ("DesignMap",),

@@ -69,8 +69,11 @@ def evolve(search: _core.PathSearch, effort: Effort, report: Report, apart: bool
 
 
 @contextmanager
-def reporter(progress: Any) -> Iterator[Report]:
-    """Yield the function to call with the part that is done and the least error so far."""
+def reporter(progress: Any, what: str = "error") -> Iterator[Report]:
+    """Yield the function to call with the part that is done and a number: the least error so far.
+
+    A bar shows `what` the number is.
+    """
     if progress is False or progress is None:
         yield _silent
     elif callable(progress):
@@ -84,7 +87,7 @@ def reporter(progress: Any) -> Iterator[Report]:
         with tqdm(total=100, unit="%", bar_format="{l_bar}{bar}| {elapsed}{postfix}") as bar:
 
             def show(part: float, best: float) -> None:
-                bar.set_postfix_str(f"error {best:.3g}", refresh=False)
+                bar.set_postfix_str(f"{what} {best:.3g}", refresh=False)
                 bar.update(int(100.0 * part) - bar.n)
 
             yield show

@@ -148,7 +148,7 @@ def fit(
         message = f"mechanism has {mechanism.driver_count} drivers: fit is for one"
         raise InputError(message)
     goals, metrics = checked_goals(mechanism, targets, timing, closed, similarity)
-    size = max([goal.radius for goal in goals if goal.in_radii], default=_drawn_size(mechanism))
+    size = max([goal.radius for goal in goals if goal.in_radii], default=drawn_size(mechanism))
     variables = checked_variables(mechanism, vary, bounds, ties, size)
     limits, must_turn = checked_limits(mechanism, where)
     goes_round = any(goal.goes_round for goal in goals) or not goals
@@ -240,7 +240,7 @@ def _assemblies(m: Mechanism) -> list[list[tuple[str, int]]]:
     ]
 
 
-def _drawn_size(m: Mechanism) -> float:
+def drawn_size(m: Mechanism) -> float:
     """Return the size of a drawing, m."""
     places = list(m.joints.values())
     sides = [max(axis) - min(axis) for axis in zip(*places, strict=True)]

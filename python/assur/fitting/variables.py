@@ -8,12 +8,10 @@ from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from assur._arrays import real_number, short, two_numbers
-from assur._validate import checked_name
+from assur._validate import checked_name, checked_names
 from assur.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from assur.kinematics.mechanism import Mechanism
 
 # Lengths without bounds, over the size of the target.
@@ -49,7 +47,7 @@ def checked_variables(m: Mechanism, vary: Any, bounds: Any, ties: Any, size: flo
     """Return the variables; errors name the dimension and say what to do."""
     known = list(m.dimensions)
     tied = _ties(m, ties)
-    names = [name for name in _matching(known, vary, "vary", "*") if name not in tied]
+    names = [name for name in matching_names(known, vary, "vary", "*") if name not in tied]
     for name, (leader, _) in tied.items():
         if leader not in names:
             message = f"ties: {name!r} follows {leader!r}, which does not vary: add it to vary"
@@ -80,14 +78,10 @@ def checked_variables(m: Mechanism, vary: Any, bounds: Any, ties: Any, size: flo
     return Variables(base, each, moving, {name: limits[name] for name in moving})
 
 
-def _matching(known: list[str], patterns: Any, what: str, default: str) -> list[str]:
+def matching_names(known: list[str], patterns: Any, what: str, default: str) -> list[str]:
     """Return the names that match one of some patterns."""
-    listed: Iterable[Any] = [default] if patterns is None else patterns
-    if isinstance(listed, str):
-        listed = [listed]
     chosen: list[str] = []
-    for pattern in listed:
-        checked_name(pattern, what)
+    for pattern in checked_names(default if patterns is None else patterns, what):
         matching = [name for name in known if fnmatchcase(name, pattern)]
         if not matching:
             message = f"{what}: {pattern!r} is no dimension, nor a pattern of some: {short(known)}"
@@ -99,7 +93,12 @@ def _matching(known: list[str], patterns: Any, what: str, default: str) -> list[
 def _ties(m: Mechanism, ties: Any) -> dict[str, tuple[str, float]]:
     """Return for every dimension that follows another one its leader and the factor."""
     found: dict[str, tuple[str, float]] = {}
-    for tie in ties:
+    try:
+        listed = list(ties)
+    except TypeError as error:
+        message = f"ties is {short(ties)}: a list of ('follower', 'leader') is needed"
+        raise InputError(message) from error
+    for tie in listed:
         if not isinstance(tie, tuple | list) or len(tie) not in (2, 3):
             message = (
                 f"ties: {short(tie)}: ('follower', 'leader') or ('follower', 'leader', factor)"
@@ -139,7 +138,7 @@ def _bounds(known: list[str], bounds: Any, size: float) -> dict[str, tuple[float
         if not low <= high:
             message = f"bounds[{pattern!r}] is ({low:g}, {high:g}): the least comes first"
             raise InputError(message)
-        for name in _matching(known, pattern, "bounds", "*"):
+        for name in matching_names(known, pattern, "bounds", "*"):
             if name.endswith(".length") and high <= 0.0:
                 message = f"bounds[{pattern!r}] is ({low:g}, {high:g}): {name!r} must be positive"
                 raise InputError(message)

@@ -94,6 +94,18 @@ class Entry:
     arrays: tuple[Any, ...]
 
 
+def front(q: npt.ArrayLike | None = None, deg: npt.ArrayLike | None = None) -> Any:
+    return assur.pareto(
+        FOUR_BAR,
+        q,
+        deg=deg,
+        maximize={"angle": assur.metric.min_transmission_angle("C"), **SWING},
+        bounds={"rocker.length": (2.3, 2.7)},
+        population=4,
+        generations=1,
+    ).designs.values
+
+
 def numbers(first: float) -> tuple[Any, ...]:
     """Numbers from the first on: one of them, in a row, in rows, and no numbers at all."""
     row = first + np.arange(4.0)
@@ -202,11 +214,15 @@ IN_DEGREES = {
         (np.array([[0.0, 2.0], [0.0, 0.5], [0.4, 0.0], [1.2, 0.2]]),),
     ),
     "assur.fit.timing": Entry(
-        lambda timing: assur.fit(
-            TRACED, {"P": [(0.0, 2.0), (0.0, 0.5), (0.4, 0.0)]}, timing=timing, evaluations=1
-        )[0].q,
+        lambda timing: (
+            assur.fit(
+                TRACED, {"P": [(0.0, 2.0), (0.0, 0.5), (0.4, 0.0)]}, timing=timing, evaluations=1
+            )[0].q
+        ),
         (np.array([0.1, 0.4, 0.7]),),
     ),
+    "assur.pareto.q": Entry(front, (np.linspace(0.0, 5.0, 6),)),
+    "assur.pareto.deg": Entry(lambda deg: front(deg=deg), (np.linspace(0.0, 300.0, 6),)),
     "assur.search.targets": Entry(
         lambda points: assur.search({"P": points}, joints=5, evaluations=1)[0].q,
         (np.array([[0.0, 2.0], [0.0, 0.5], [0.4, 0.0], [1.2, 0.2]]),),

@@ -48,6 +48,8 @@ NOT_CALLED = {
         "Limits",
         "Measures",
         "Motion",
+        "ParetoFront",
+        "ParetoFront.__getitem__",
         "Remedy",
         "Run",
         "Sensitivity",

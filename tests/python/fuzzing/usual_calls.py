@@ -325,6 +325,23 @@ def _of_searches() -> Iterable[tuple[str, Call]]:
     yield from named("Fits", found, resume=few, save={"folder": "found"})
 
 
+def _of_fronts() -> Iterable[tuple[str, Call]]:
+    goals = {"stroke": metric.span("bore"), "angle": metric.min_transmission_angle("B")}
+    given: dict[str, Any] = {
+        "mechanism": assur.SliderCrank(0.1, 0.4),
+        "q": TURN,
+        "maximize": goals,
+        "bounds": {"crank.length": (0.05, 0.2)},
+        "population": 4,
+        "generations": 2,
+        "time_limit": 0.5,
+    }
+    yield "pareto", call(assur.pareto, **given)
+    front = assur.pareto(**given)
+    page = {"path": "front.html"}
+    yield from named("ParetoFront", front, plot={}, to_html=page)
+
+
 def _of_parts() -> Iterable[tuple[str, Call]]:
     rows: dict[str, Any] = {"q": [0.0, 1.0], "value": [1.0, 1.0]}
     shaft = {"link": "crank", "torque": 1.0, "stiffness": 1.0, "damping": 1.0}
@@ -468,6 +485,7 @@ def usual_calls() -> dict[str, Call]:
         _of_machines,
         _of_sweeps,
         _of_searches,
+        _of_fronts,
         _of_parts,
         _of_modules,
     )

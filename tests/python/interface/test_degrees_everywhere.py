@@ -40,6 +40,16 @@ CALLS: dict[str, Callable[..., Any]] = {
     "Machine.reduced_inertia": lambda **at: MACHINE.reduced_inertia(**at).value,
     "Machine.reduced_moment": MACHINE.reduced_moment,
     "Machine.potential": MACHINE.potential,
+    "pareto": lambda **at: (
+        assur.pareto(
+            FOUR_BAR,
+            maximize={"angle": assur.metric.min_transmission_angle("C"), **SWING},
+            bounds={"rocker.length": (2.3, 2.7)},
+            population=4,
+            generations=2,
+            **at,
+        ).designs.values
+    ),
     "sweep": lambda **at: assur.sweep(FOUR_BAR, {}, **at, metrics=SWING)["swing"],
 }
 ONE: dict[str, Callable[..., Any]] = {

@@ -28,6 +28,7 @@ RESULTS = {
         "Limits",
         "Measures",
         "Motion",
+        "ParetoFront",
         "Remedy",
         "Run",
         "Sensitivity",
@@ -79,6 +80,7 @@ READ_IN_PLACE = {
     "Motion.explain": 1,
     "Motion.instant_centre": 1,
     "Motion.plot": 1,
+    "ParetoFront.plot": 2,
     "Run.at": 1,
     "Run.plot": 1,
     "Runs.at": 1,
@@ -101,6 +103,7 @@ READ_IN_PLACE = {
     "flywheel.Flywheel.work": 1,
     "flywheel.from_table": 1,
     "metric.deviation": 1,
+    "pareto": 1,
     "pictures.centrodes": 1,
     "slider_crank.plot_convergence": 1,
     "slider_crank.plot_deviation": 2,
@@ -124,6 +127,7 @@ OTHER_DEFAULTS: dict[tuple[str, str], Any] = {
     ("Mechanism.solve", "order"): 2,  # what most users ask for
     ("Mechanism.to_html", "dark"): None,  # as the reader's browser has it
     ("Motion.to_html", "dark"): None,
+    ("ParetoFront.to_html", "dark"): None,
     ("Run.to_html", "dark"): None,
     ("kinematics.timed.TimedMotion.to_html", "dark"): None,
     ("pictures.hodograph", "order"): 1,  # of velocities

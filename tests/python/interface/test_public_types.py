@@ -31,6 +31,8 @@ WIDE = {
     "fit(progress)": "the same",
     "fit(targets)": "points, pairs of arrays, or classes of assur.target: each is checked",
     "fit(ties)": "names, and a number that may follow",
+    "pareto(progress)": "the same",
+    "pareto(ties)": "names, and a number that may follow",
     "search(progress)": "the same",
     "sweep(progress)": "the same",
 }

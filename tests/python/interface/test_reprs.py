@@ -132,6 +132,21 @@ def curve() -> assur.ConfigurationCurve:
     return assur.examples.klann_leg().configuration_curve()
 
 
+@functools.cache
+def front() -> assur.ParetoFront:
+    return assur.pareto(
+        assur.SliderCrank(0.1, 0.4),
+        Q[:9],
+        minimize={
+            f"the greatest position {k} of the piston": assur.metric.max("bore") for k in range(9)
+        },
+        maximize={"angle": assur.metric.min_transmission_angle("B")},
+        bounds={"*.length": (0.1, 0.4)},
+        population=8,
+        generations=2,
+    )
+
+
 # By the names of classes, those of what results hold after a dot.
 MADE: dict[str, Callable[[], object]] = {
     "Analogues": lambda: motion().joint("C"),
@@ -182,6 +197,7 @@ MADE: dict[str, Callable[[], object]] = {
     "Mechanism.find": lambda: assur.SliderCrank(0.1, 0.4).find("bore", 0.4),
     "Mechanism.follow": lambda: chain(20).follow(laws.Uniform(0.0, 0.1, 1.0), Q / 10.0),
     "Motion": lambda: chain(20).solve(0.01 * Q[:9]),
+    "ParetoFront": front,
     "Pressure": lambda: assur.Pressure("bore", 0.01, long_table(), "forward"),
     "Remedy": lambda: refusal().remedies[0],
     "Run": run,

@@ -175,6 +175,26 @@ def test_search(tmp_path: Path) -> None:
     assert_type(fits[0].report(), str)
 
 
+def test_pareto(tmp_path: Path) -> None:
+    front = assur.pareto(
+        four_bar(),
+        np.linspace(0.0, 6.0, 13),
+        minimize={"swing": assur.metric.span("rocker")},
+        maximize={"angle": assur.metric.min_transmission_angle("C")},
+        where=[assur.metric.reachable()],
+        bounds={"coupler.length": (4.0, 4.6)},
+        population=4,
+        generations=2,
+    )
+    assert_type(front, assur.ParetoFront)
+    assert_type(front[0], assur.Mechanism)
+    assert_type(front.designs, assur.Mechanism)
+    assert_type(front.values["swing"], npt.NDArray[np.float64])
+    assert_type(front.plot("swing", "angle"), Axes)
+    front.to_html(tmp_path / "front.html")
+    assert len(front) >= 1
+
+
 def test_sweep(tmp_path: Path) -> None:
     m, q = four_bar(), np.linspace(0.0, 6.0, 13)
     found = assur.sweep(

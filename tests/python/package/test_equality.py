@@ -262,6 +262,7 @@ RESULTS = {
     "Limits",
     "Measures",
     "Motion",
+    "ParetoFront",
     "Remedy",
     "Run",
     "Runs",

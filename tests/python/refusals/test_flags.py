@@ -95,6 +95,21 @@ def found() -> Any:
 
 
 @cache
+def front() -> Any:
+    return fronts()
+
+
+def fronts(**options: Any) -> Any:
+    goals = {"swing": metric.span("rocker"), "angle": metric.min_transmission_angle("C")}
+    few: dict[str, Any] = {
+        "bounds": {"rocker.length": (2.4, 2.6)},
+        "population": 4,
+        "generations": 1,
+    }
+    return assur.pareto(WHEEL, [0.0, 1.0, 2.0], maximize=goals, **few, **options)
+
+
+@cache
 def design_map() -> Any:
     both = {"rocker.length": [2.4, 2.6], "coupler.length": [2.9, 3.1]}
     return WHEEL.map("assemblies", both)
@@ -136,6 +151,9 @@ CALLS: dict[str, Callable[..., Any]] = {
     "DesignMap.plot": lambda _, **f: design_map().plot(**f),
     "SingularLocus.plot": lambda _, **f: loci()[0].plot("C", **f),
     "Workspace.plot": lambda _, **f: workspace().plot(**f),
+    "pareto": lambda _, **f: fronts(**f),
+    "ParetoFront.plot": lambda _, **f: front().plot(**f),
+    "ParetoFront.to_html": lambda at, **f: front().to_html(at / "f", **f),
     "Run.plot": lambda _, **f: RUN.plot(**f),
     "Run.to_html": lambda at, **f: RUN.to_html(at / "r", **f),
     "Tabular.to_dataframe": lambda _, **f: RUN.to_dataframe(**f),

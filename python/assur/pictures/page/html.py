@@ -57,7 +57,7 @@ def write_page(
         raise InputError(message)
     if dark is not None:
         dark = flag(dark, "dark")
-    played, data = _contents(of, q, speed, duration, joint, diagrams)
+    played, data = contents(of, q, speed, duration, joint, diagrams)
     data["title"] = out.stem if title is None else title
     text = page(played, data, dark)
     with writing(out):
@@ -70,7 +70,7 @@ def notebook_html(of: Mechanism | Motion | Turn) -> str | None:
     None where there is nothing to play: the notebook then shows the repr.
     """
     try:
-        played, data = _contents(of)
+        played, data = contents(of)
     except AssurError:
         return None
     identifier = f"assur-{uuid4().hex}"
@@ -96,26 +96,36 @@ mount(root, {_json(data)});
 def notebook_svg(of: Mechanism | Motion) -> str | None:
     """Return the static picture alone."""
     try:
-        return svg_picture(_contents(of)[0])
+        return svg_picture(contents(of)[0])
     except AssurError:
         return None
 
 
 def page(played: Played, data: dict[str, Any], dark: bool | None) -> str:
-    """Return the page: nothing in it comes from elsewhere, and nothing can be fetched."""
+    """Return the page of one mechanism."""
     start = (
         f"{script()}\n"
         'window.assurPage = mount(document.getElementById("assur"), '
         'JSON.parse(document.getElementById("assur-data").textContent));\n'
     )
     style = f"html,body{{height:100%;margin:0}}\n{css()}"
-    picture = svg_picture(played, own_style=False)
+    body = f"""<main id="assur" class="assur"{theme(dark)}>
+{svg_picture(played, own_style=False)}
+</main>"""
+    return document(data["title"], style, body, data, start)
+
+
+def theme(dark: bool | None) -> str:
+    """Return the attribute of an element that is dark or light, not as the reader's system."""
+    return "" if dark is None else f' data-theme="{"dark" if dark else "light"}"'
+
+
+def document(title: str, style: str, body: str, data: Any, start: str) -> str:
+    """Return a document: nothing in it comes from elsewhere, and nothing can be fetched."""
     policy = (
         f"default-src 'none'; script-src {_hash(start)}; style-src {_hash(style)}; img-src data:; "
         "base-uri 'none'; form-action 'none'"
     )
-    theme = "" if dark is None else f' data-theme="{"dark" if dark else "light"}"'
-    title = html.escape(data["title"])
     return f"""<!doctype html>
 <html lang="en">
 <head>
@@ -123,13 +133,11 @@ def page(played: Played, data: dict[str, Any], dark: bool | None) -> str:
 <meta http-equiv="Content-Security-Policy" content="{policy}">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="generator" content="assur">
-<title>{title}</title>
+<title>{html.escape(title)}</title>
 <style>{style}</style>
 </head>
 <body>
-<main id="assur" class="assur"{theme}>
-{picture}
-</main>
+{body}
 <script id="assur-data" type="application/json">{_json(data)}</script>
 <script type="module">{start}</script>
 </body>
@@ -156,7 +164,7 @@ def _variables(style: Style, panel: dict[str, str]) -> str:
     return "".join(f"--{name}:{colour};" for name, colour in colours.items())
 
 
-def _contents(
+def contents(
     of: Mechanism | Motion | Turn,
     q: Any = None,
     speed: Any = None,
@@ -164,6 +172,7 @@ def _contents(
     joint: Any = None,
     diagrams: Any = None,
 ) -> tuple[Played, dict[str, Any]]:
+    """Return what a page plays, and its numbers; errors name the argument."""
     if speed is not None:
         speed = real_number(speed, "speed")
     if duration is not None:
