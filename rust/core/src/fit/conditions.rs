@@ -9,8 +9,8 @@ use crate::sweep::Metric;
 
 /// Limits are narrowed by this part of their unit: positions of the travel may miss an extreme by as much. A limit
 /// counts as kept if it is missed by less than that.
-const MARGIN: f64 = 5e-5;
-pub(super) const KEPT: f64 = 4e-5;
+const MARGIN: f64 = 2e-4;
+pub(super) const KEPT: f64 = 1.9e-4;
 
 /// What a metric is to be.
 #[derive(Debug, Clone, Copy, PartialEq)]

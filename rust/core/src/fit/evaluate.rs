@@ -144,7 +144,34 @@ impl Problem<'_> {
         Ok(all)
     }
 
-    /// Solves designs of one assembly over a whole turn, or over given coordinates.
+    /// Solves points of one assembly at the positions of their targets.
+    pub(super) fn at_positions(
+        &self,
+        points: &mut [&mut Point],
+        assembly: usize,
+        cancel: &AtomicBool,
+    ) -> Result<Motion, SolveError> {
+        let designs = points.len();
+        let mut dimensions = vec![0.0; designs * self.mechanism.dimensions().len()];
+        let mut q = Vec::with_capacity(designs * self.positions());
+        for (design, point) in points.iter_mut().enumerate() {
+            self.set_timing(point);
+            self.variables.write(&point.x, &mut dimensions, (design, designs));
+            q.extend_from_slice(&point.q);
+        }
+        self.mechanism.solve_with(
+            &Request {
+                dimensions: &dimensions,
+                coordinates: Coordinates::PerDesign(&q),
+                signs: &self.assemblies[assembly],
+                order: 0,
+                outputs: &self.outputs,
+            },
+            &self.control(cancel),
+        )
+    }
+
+    /// Solves designs of one assembly over a whole turn.
     pub(super) fn curves(
         &self,
         dimensions: &[f64],

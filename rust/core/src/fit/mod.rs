@@ -17,6 +17,7 @@ mod residuals;
 mod start;
 mod step;
 pub(crate) mod target;
+mod turned;
 pub(crate) mod variables;
 
 #[cfg(test)]

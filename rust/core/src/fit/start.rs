@@ -11,6 +11,7 @@ use super::place::{Placed, Placer};
 use super::point::Point;
 use super::problem::{Problem, TRAVEL_POSITIONS, Travel, is_solved};
 use super::target::{FitTarget, Freedom, Timing, within_half_turn};
+use super::turned::turn_bodies;
 use crate::batch::request::Motion;
 use crate::description::dimension::Dimension;
 use crate::description::error::SolveError;
@@ -84,6 +85,10 @@ impl<'p> Starts<'p> {
         for assembly in 0..self.problem.assemblies.len() {
             let of = starts.iter_mut().filter(|start| start.0 == assembly);
             let mut points: Vec<&mut Point> = of.map(|start| &mut start.1).collect();
+            if points.is_empty() {
+                continue;
+            }
+            turn_bodies(&self.problem, &mut points, assembly, cancel)?;
             self.problem.evaluate(&mut points, (assembly, TRAVEL_POSITIONS), cancel)?;
         }
         starts.retain(|start| start.1.value.is_finite());
