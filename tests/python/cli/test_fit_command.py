@@ -53,9 +53,10 @@ def test_a_path() -> None:
     assert repr(wanted) in done.out
     files = sorted(Path("new/legs").iterdir())
     assert [str(file) for file in files] == done.out.splitlines()[-len(files) :]
-    assert [dict(assur.load(file).dimensions) for file in files] == [
-        dict(fit.mechanism.dimensions) for fit in wanted
-    ]
+    for file, fit in zip(files, wanted, strict=True):
+        loaded = assur.load(file)
+        assert isinstance(loaded, assur.Mechanism)
+        assert dict(loaded.dimensions) == dict(fit.mechanism.dimensions)
 
 
 def test_a_function_poses_and_timing() -> None:

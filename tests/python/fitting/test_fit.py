@@ -246,7 +246,9 @@ def test_it_goes_on_copies_and_writes(tmp_path: Path) -> None:
     assert again[0].mechanism == found[0].mechanism
     assert copy.copy(found)[0].error == found[0].error
     file = found.save(tmp_path)[0]
-    assert dict(assur.load(file).dimensions) == dict(found[0].mechanism.dimensions)
+    loaded = assur.load(file)
+    assert isinstance(loaded, assur.Mechanism)
+    assert dict(loaded.dimensions) == dict(found[0].mechanism.dimensions)
 
 
 REFUSED: dict[str, tuple[dict[str, Any], str]] = {

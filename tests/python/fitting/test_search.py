@@ -32,17 +32,17 @@ TURN = np.linspace(0.0, 2.0 * np.pi, 5001)
 
 
 @functools.cache
-def hook() -> assur.Fits:
+def hook() -> assur.Fits[assur.LinkageFit]:
     return assur.search({"P": HOOK}, evaluations=1)
 
 
 @functools.cache
-def egg() -> assur.Fits:
+def egg() -> assur.Fits[assur.LinkageFit]:
     return assur.search({"foot": EGG}, closed=True, joints=9, evaluations=1)
 
 
 @functools.cache
-def letter(name: str) -> assur.Fits:
+def letter(name: str) -> assur.Fits[assur.LinkageFit]:
     return assur.search({"P": path(name)}, evaluations=40_000, threads=2)
 
 

@@ -86,12 +86,12 @@ def measures() -> assur.Measures:
 
 
 @functools.cache
-def searched() -> assur.Fits:
+def searched() -> assur.Fits[assur.LinkageFit]:
     return assur.search({"the_traced_joint_of_the_path": HOOK}, evaluations=1)
 
 
 @functools.cache
-def fitted() -> assur.Fits:
+def fitted() -> assur.Fits[assur.DesignFit]:
     four_bar = assur.FourBar(1.0, 3.0, 2.5, 3.0, point=(1.5, 1.0))
     return assur.fit(four_bar, {"P": HOOK}, evaluations=1)
 

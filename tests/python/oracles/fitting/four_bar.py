@@ -34,7 +34,7 @@ def transmission(dimensions: Mapping[str, Any], sign: int, q: Any) -> npt.NDArra
     at = moved(dimensions, sign, q)
     d = complex(dimensions["ground.D.x"], dimensions["ground.D.y"])
     cosine = np.real(at["axis"] * np.conj((at["C"] - d) / dimensions["rocker.length"]))
-    return np.arccos(np.abs(cosine))
+    return np.asarray(np.arccos(np.abs(cosine)))
 
 
 def turns(dimensions: Mapping[str, Any]) -> bool:
