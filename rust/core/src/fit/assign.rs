@@ -87,7 +87,8 @@ pub(super) fn missed(target: &FitTarget, k: usize, motion: &Motion, row: usize) 
         let values = &series(motion, number.quantity)?.derivatives[0];
         let missed = values[row * width + number.axis.min(width - 1)] - number.wanted[k];
         let missed = if number.is_angle { within_half_turn(missed) } else { missed };
-        Some((number.weight * missed).powi(2))
+        let missed = number.weight * missed;
+        Some(missed * missed)
     };
     let sum: f64 = target.numbers.iter().filter_map(of).sum();
     if sum.is_nan() { f64::INFINITY } else { sum }

@@ -27,7 +27,7 @@ impl Course {
             Vector::new(points[2 * row], points[2 * row + 1])
         };
         let is_solved_at =
-            |place: usize| is_solved(&motion.status[rows.start + place % TRAVEL_POSITIONS]);
+            |place: usize| is_solved(motion.status[rows.start + place % TRAVEL_POSITIONS]);
         if (0..TRAVEL_POSITIONS).all(is_solved_at) {
             return Some(Self { points: (0..TRAVEL_POSITIONS).map(at).collect(), stretch: None });
         }
@@ -78,7 +78,7 @@ mod tests {
     fn the_longest_stretch_passes_the_end_of_the_turn() {
         let is_solved = |place: usize| {
             let place = place % TRAVEL_POSITIONS;
-            place < 10 || place > 60 || (20..30).contains(&place)
+            !(10..=60).contains(&place) || (20..30).contains(&place)
         };
         assert_eq!(longest(is_solved), Some((61, 12)));
         assert_eq!(longest(|place| place % TRAVEL_POSITIONS < 5), None);

@@ -140,13 +140,13 @@ impl Fit {
         for (target, positions, extra) in problem.parts() {
             let numbers = &point.x[extra + target.extra() - target.freedom.numbers()..]
                 [..target.freedom.numbers()];
-            if let (Freedom::Place, Some(place)) = (target.freedom, Placing::of_place(numbers)) {
-                if let Some(moved) = place.dimensions(&problem, &dimensions) {
-                    dimensions = moved;
-                    if drives_from_the_frame(mechanism) {
-                        for q in &mut q[positions] {
-                            *q = place.coordinate(*q);
-                        }
+            if let (Freedom::Place, Some(place)) = (target.freedom, Placing::of_place(numbers))
+                && let Some(moved) = place.dimensions(&problem, &dimensions)
+            {
+                dimensions = moved;
+                if drives_from_the_frame(mechanism) {
+                    for q in &mut q[positions] {
+                        *q = place.coordinate(*q);
                     }
                 }
             }
@@ -214,7 +214,7 @@ impl Fit {
         for (assembly, point) in starts {
             match blocks.last_mut() {
                 Some((same, block)) if *same == assembly && block.len() < SIDE_BY_SIDE => {
-                    block.push(point)
+                    block.push(point);
                 }
                 _ => blocks.push((assembly, vec![point])),
             }

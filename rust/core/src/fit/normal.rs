@@ -46,7 +46,7 @@ impl Rows {
                 *along += self.by_q[k] * derivative;
             }
         }
-        let follow = &mut normal.follow[position * (1 + width)..][..1 + width];
+        let follow = &mut normal.follow[position * (1 + width)..][..=width];
         follow[0] = -own / square;
         for i in 0..width {
             let share = self.along[i] / square;

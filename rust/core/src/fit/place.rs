@@ -76,8 +76,6 @@ impl Placing {
                     let x = kinds.iter().position(|&kind| kind == Dimension::GroundX { joint })?;
                     self.point(Vector::new(dimensions[x], value)).y
                 }
-                Dimension::Length { .. } | Dimension::JointX { .. } => size * value,
-                Dimension::JointY { .. } | Dimension::SlideOffset { .. } => side * size * value,
                 Dimension::SlideAngle { slide } if linkage.slides[slide].on == linkage.ground => {
                     side * value + self.by.angle()
                 }
@@ -87,8 +85,12 @@ impl Placing {
                 {
                     return None;
                 }
-                Dimension::SlideOriginX { .. } => size * value,
-                Dimension::SlideOriginY { .. } => side * size * value,
+                Dimension::Length { .. }
+                | Dimension::JointX { .. }
+                | Dimension::SlideOriginX { .. } => size * value,
+                Dimension::JointY { .. }
+                | Dimension::SlideOffset { .. }
+                | Dimension::SlideOriginY { .. } => side * size * value,
             };
         }
         Some(moved)
@@ -212,7 +214,7 @@ impl Placer {
             let middle = mean(&at);
             let (mut product, mut square) = (Vector::ZERO, 0.0);
             for (&point, &at) in points.iter().zip(&at) {
-                product = product + (point - target_mean) * (at - middle).conj();
+                product += (point - target_mean) * (at - middle).conj();
                 square += (at - middle).norm2();
             }
             if turns_back {

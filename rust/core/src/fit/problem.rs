@@ -165,8 +165,8 @@ pub(super) fn between(q: &[f64], count: usize) -> Vec<f64> {
 }
 
 /// Whether a position is solved with its analogues.
-pub(super) fn is_solved(status: &u8) -> bool {
-    *status <= Status::NearSingular as u8
+pub(super) fn is_solved(status: u8) -> bool {
+    status <= Status::NearSingular as u8
 }
 
 fn outputs(quantities: impl Iterator<Item = Quantity>) -> Outputs {

@@ -22,7 +22,7 @@ pub(super) fn linearize(problem: &Problem, solved: &Solved, design: usize, point
     let first = design * all;
     point.normal.clear(point.x.len(), all);
     point.value = 0.0;
-    if !solved.status[first..first + all].iter().all(is_solved) {
+    if !solved.status[first..first + all].iter().copied().all(is_solved) {
         point.value = f64::INFINITY;
         return;
     }

@@ -60,7 +60,7 @@ impl<'p> Starts<'p> {
         let mut starts = vec![];
         for (design, x) in designs.into_iter().enumerate() {
             let rows = design * TRAVEL_POSITIONS..(design + 1) * TRAVEL_POSITIONS;
-            let moves = motion.status[rows.clone()].iter().all(is_solved);
+            let moves = motion.status[rows.clone()].iter().copied().all(is_solved);
             if problem.travel == Travel::WholeTurn && !moves {
                 continue;
             }
@@ -118,7 +118,7 @@ impl<'p> Starts<'p> {
                 };
             }
             if low.is_finite() && high.is_finite() {
-                return if is_bar && low > 0.0 && index % 2 == 0 {
+                return if is_bar && low > 0.0 && index.is_multiple_of(2) {
                     random.log_between(low, high)
                 } else {
                     random.between(low, high)

@@ -98,8 +98,10 @@ impl FitTarget {
     pub(super) fn size(&self) -> f64 {
         let of = |number: &TargetNumber| -> f64 {
             let mean = number.wanted.iter().sum::<f64>() / number.wanted.len() as f64;
-            let square =
-                |(wanted, weight): (&f64, &f64)| (number.weight * weight * (wanted - mean)).powi(2);
+            let square = |(wanted, weight): (&f64, &f64)| {
+                let off = number.weight * weight * (wanted - mean);
+                off * off
+            };
             number.wanted.iter().zip(&self.weights).map(square).sum()
         };
         self.numbers.iter().map(of).sum()
