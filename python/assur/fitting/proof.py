@@ -92,7 +92,7 @@ def _distance(motion: Motion, joint: str, target: PathTarget) -> Float:
 def _greatest(
     mechanism: Mechanism, q: Float, height: Callable[[Motion], Float], heights: Float
 ) -> float:
-    """Return the greatest height over a turn: narrowed about the greatest of those at q."""
+    """Return the greatest height over a travel: narrowed about the greatest of those at q."""
     best = int(heights.argmax())
     step = q[1] - q[0]
 
@@ -100,5 +100,8 @@ def _greatest(
         return height(mechanism.solve(tried.ravel(), order=0)).reshape(tried.shape)
 
     low, high = np.array([q[best] - step]), np.array([q[best] + step])
+    if not np.isclose(q[-1] + step - q[0], 2.0 * np.pi):
+        # A travel that is no whole turn has ends.
+        low, high = np.maximum(low, q[0]), np.minimum(high, q[-1])
     tried, _ = narrowed(at, low, high, PLACES, CLOSEST)
     return max(float(at(tried).max()), float(heights[best]))

@@ -148,7 +148,7 @@ fn free_coordinates_go_to_the_nearest_places() {
     };
     let compiled = Compiled::new(request(&mechanism, vec![target], vec![]));
     let mut at = point(&compiled, &mechanism, vec![1.0, 2.0]);
-    for _ in 0..20 {
+    for _ in 0..300 {
         value(&compiled, &mechanism, &mut at);
         let width = 1 + at.x.len();
         for k in 0..2 {
