@@ -17,9 +17,12 @@ from assur.fitting.goals import checked_goals, metric_unit
 from assur.fitting.limits import checked_limits, guards, taken
 from assur.fitting.variables import checked_variables
 from assur.fitting.wanted import MOST_SEED
+from assur.kinematics.model import MechanismModel
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
+
+    import numpy.typing as npt
 
     from assur.fitting.design import DesignFit
     from assur.fitting.effort import Effort, Progress
@@ -42,7 +45,7 @@ def fit(
     bounds: Mapping[str, tuple[float, float]] | None = None,
     ties: Iterable[tuple[Any, ...]] = (),
     where: Iterable[Condition] = (),
-    timing: Any = None,
+    timing: npt.ArrayLike | None = None,
     closed: bool | None = None,
     similarity: bool | str = False,
     full_rotation: bool | None = None,
@@ -141,6 +144,10 @@ def fit(
     >>> found[0].error < 0.01
     True
     """
+    given: object = mechanism
+    if not isinstance(given, MechanismModel):
+        message = f"mechanism is {short(given)}: a Mechanism is needed"
+        raise InputError(message)
     if mechanism.shape:
         message = f"mechanism is a batch of designs {mechanism.shape}: one design is needed"
         raise InputError(message)

@@ -118,7 +118,8 @@ def _path(m: Mechanism, name: str, path: Path) -> Goal:
     weights = _weights(path.weights, path.weight, len(points), what)
     when, q = _timing(path.timing, path.phase, path.ordered, len(points), what)
     free = {False: "none", True: "similarity", "place": "place"}
-    if path.similarity not in (False, True, "place"):
+    asked: object = path.similarity
+    if not isinstance(asked, bool | str) or asked not in free:
         message = f"similarity is {short(path.similarity)}: True, False or 'place' is needed"
         raise InputError(message)
     numbers: list[Number] = [

@@ -12,8 +12,10 @@ Path(4 points, closed)
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING, Literal
+
+from assur._summary import shortened
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -21,6 +23,9 @@ if TYPE_CHECKING:
     from assur.sweeps.terms import Metric
 
 __all__ = ["Function", "Near", "Path", "Poses"]
+
+# Of a metric that is a long sum.
+MOST_LETTERS = 90
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -55,6 +60,7 @@ class Path:
     """
 
     points: npt.ArrayLike
+    _: KW_ONLY
     timing: npt.ArrayLike | None = None
     phase: bool = False
     ordered: bool = True
@@ -99,6 +105,7 @@ class Function:
 
     coordinate: npt.ArrayLike
     value: npt.ArrayLike
+    _: KW_ONLY
     phase: bool = False
     offset: bool = False
     scale: bool = False
@@ -140,6 +147,7 @@ class Poses:
     """
 
     poses: npt.ArrayLike
+    _: KW_ONLY
     timing: npt.ArrayLike | None = None
     phase: bool = False
     turned: bool = False
@@ -151,7 +159,7 @@ class Poses:
         return f"Poses({_count(self.poses)} poses)"
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Near:
     """A value that a metric is to be near.
 
@@ -168,12 +176,16 @@ class Near:
     --------
     >>> from assur import metric, target
     >>> target.Near(metric.span("B.x"), 0.1)
-    Near(metric=span('B.x'), value=0.1, unit=None)
+    Near(span('B.x'), 0.1)
     """
 
     metric: Metric
     value: float
+    _: KW_ONLY
     unit: float | None = None
+
+    def __repr__(self) -> str:
+        return f"Near({shortened(repr(self.metric), MOST_LETTERS)}, {self.value!r})"
 
 
 def _count(rows: object) -> int | str:

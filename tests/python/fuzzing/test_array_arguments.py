@@ -186,6 +186,7 @@ OPTIONAL = (
     "Machine.d_acceleration.effort",
     "Machine.linearize.effort",
     "Machine.step.atol",
+    "assur.fit.timing",
     "Machine.step.effort",
     "Mechanism.map.deg",
     "Mechanism.with_driver.deg",

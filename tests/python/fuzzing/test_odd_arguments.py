@@ -42,10 +42,12 @@ RESULTS = (Bearing, Extremes, Reactions, TimedMotion)
 NOT_CALLED = {
     *("Analogues", "Assemblies", "ConfigurationCurve", "DeadPoint", "Defect", "DesignMap", "Group"),
     *(
+        "DesignFit",
         "Fit",
         "Fits",
         "Fits.__getitem__",
         "Limits",
+        "LinkageFit",
         "Measures",
         "Motion",
         "ParetoFront",

@@ -99,7 +99,8 @@ def test_calls_with_coordinates_take_degrees() -> None:
     }
     # What holds coordinates beside values, as a record or a table does, or goes on from them.
     records = {
-        "DeadPoint", "Fit", "Machine.step", "Mechanism.defects", "SingularLocus", "Table",
+        "DeadPoint", "DesignFit", "Fit", "LinkageFit", "Machine.step", "Mechanism.defects",
+        "SingularLocus", "Table",
         "balance.fit", "balance.harmonics", "balance.rotating_parts", "events.Position",
         "flywheel.Extreme", "slider_crank.Extreme",
     }  # fmt: skip

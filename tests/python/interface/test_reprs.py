@@ -250,6 +250,10 @@ MADE: dict[str, Callable[[], object]] = {
     ),
     "adapters.scipy.StateEquations": lambda: assur.adapters.scipy.StateEquations(press()),
     "metric.Metric": sum_of_metrics,
+    "target.Function": lambda: assur.target.Function(np.zeros(50), np.zeros(50)),
+    "target.Near": lambda: assur.target.Near(sum_of_metrics(), 1.0),
+    "target.Path": lambda: assur.target.Path(np.zeros((50, 2)), timing=np.zeros(50)),
+    "target.Poses": lambda: assur.target.Poses(np.zeros((50, 3))),
     "slider_crank.Deviation": lambda: assur.slider_crank.deviation(np.linspace(0.1, 0.3, 99), 2),
 }
 # Classes of a few numbers and names: nothing in them is long.

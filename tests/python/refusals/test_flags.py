@@ -186,6 +186,9 @@ CALLS: dict[str, Callable[..., Any]] = {
         evaluations=1,
         **f,
     ),
+    "path_error": lambda _, **f: metric.path_error(
+        "P", [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)], kind="chamfer", **f
+    ),
     "LinkageFit.plot": lambda _, **f: found()[0].plot(**f),
     "Fits.resume": lambda _, **f: found().resume(**f),
 }

@@ -183,7 +183,11 @@ class Runs(Sequence[Run]):
         >>> machine.run(t_end=1.0, q0=[0.0, 1.0], speed0=3.0).explain(1)
         'reached its end'
         """
-        outcome = self._outcome(index)
+        try:
+            outcome = self._outcome(index)
+        except IndexError as error:
+            message = f"explain({short(index)}): there is no such run in {self.shape}"
+            raise InputError(message) from error
         return str(outcome) if isinstance(outcome, AssurError) else self[index].message
 
     def _outcome(self, index: int | tuple[int, ...]) -> _core.Run | AssurError:
