@@ -13,8 +13,6 @@ from assur.sweeps.measuring import located
 from assur.sweeps.terms import Condition, FullRotation, Leaf, Metric
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from assur.kinematics.mechanism import Mechanism
 
 # The least transmission angle where none is asked for, rad, and what counts as a miss of 1.
@@ -47,7 +45,11 @@ def checked_limits(m: Mechanism, where: Any) -> tuple[list[Limit], bool]:
     """Return the conditions, and whether one of them asks for a full turn."""
     limits: list[Limit] = []
     must_turn = False
-    listed: Iterable[Any] = [where] if isinstance(where, Condition) else where
+    try:
+        listed = [where] if isinstance(where, Condition) else list(where)
+    except TypeError as error:
+        message = f"where is {short(where)}: a list of conditions is needed"
+        raise InputError(message) from error
     for condition in listed:
         if not isinstance(condition, Condition):
             message = (
