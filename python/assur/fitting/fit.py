@@ -13,7 +13,7 @@ from assur.errors import AssurWarning, InputError
 from assur.fitting.designs import Asked, measured_designs, no_design
 from assur.fitting.effort import checked_effort, reporter
 from assur.fitting.fits import Fits
-from assur.fitting.goals import checked_goals, metric_unit
+from assur.fitting.goals import checked_goals
 from assur.fitting.limits import checked_limits, guards, taken
 from assur.fitting.variables import checked_variables
 from assur.fitting.wanted import MOST_SEED
@@ -179,8 +179,8 @@ def fit(
         [
             *(limit.parts for limit in (*limits, *guards(mechanism, limits))),
             *(
-                (taken(mechanism, near.metric), "near", near.value, metric_unit(name, near))
-                for name, near in metrics.items()
+                (taken(mechanism, near.metric), "near", near.value, near.unit or 1.0)
+                for near in metrics.values()
             ),
         ],
         [[sign for _, sign in assembly] for assembly in asked.assemblies],

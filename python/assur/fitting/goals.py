@@ -65,8 +65,7 @@ def checked_goals(
     for name, target in targets.items():
         checked_name(name, "targets")
         if isinstance(target, Near):
-            metric_unit(str(name), target)
-            metrics[str(name)] = target
+            metrics[str(name)] = _near(str(name), target)
             continue
         known = _known(m, name, target)
         if isinstance(known, Path):
@@ -255,17 +254,17 @@ def _timing(
     return ("phase" if flag(phase, "phase") else "fixed"), q.tolist()
 
 
-def metric_unit(name: str, target: Near) -> float:
-    """Return what counts as a miss of 1 of a metric's target."""
+def _near(name: str, target: Near) -> Near:
+    """Return the target of a metric, with its unit: what counts as a miss of 1."""
     metric: object = target.metric
     if not isinstance(metric, Metric):
         message = f"targets[{name!r}]: {short(metric)} is no metric"
         raise InputError(message)
     value = real_number(target.value, f"targets[{name!r}]")
     if target.unit is None:
-        return abs(value) or 1.0
+        return Near(metric, value, unit=abs(value) or 1.0)
     unit = not_negative(target.unit, f"targets[{name!r}]: unit")
     if unit == 0.0:
         message = f"targets[{name!r}]: unit is 0: a positive one is needed"
         raise InputError(message)
-    return unit
+    return Near(metric, value, unit=unit)

@@ -70,7 +70,7 @@ class Path:
     weights: npt.ArrayLike | None = None
 
     def __repr__(self) -> str:
-        closed = ", closed" if self.closed else ""
+        closed = ", closed" if self.closed is True else ""
         timing = ", with timing" if self.timing is not None else ""
         return f"Path({_count(self.points)} points{closed}{timing})"
 
