@@ -105,22 +105,90 @@ fn gradients_of_means() {
     assert!((found.values[1][0] - root).abs() < 1e-13);
 }
 
+/// Gradients of metrics that one position decides, and of what is made of them, beside central differences.
+fn assert_gradients(mechanism: &Mechanism, metrics: &[&dyn Metric]) {
+    // Not the same on both sides of a dead point: there two positions would decide.
+    let q: Vec<f64> = turn(89).iter().map(|q| q + 0.013).collect();
+    let drawing = mechanism.drawing();
+    let by: Vec<usize> = (0..drawing.len()).collect();
+    let of: Vec<usize> = (0..metrics.len()).collect();
+    let measure = |dimensions: &[f64]| {
+        let gradients = Gradients { of: &of, by: &by };
+        let sweep = Sweep { metrics, gradients, ..Sweep::of(mechanism, dimensions, &q) };
+        let found = mechanism.measure(&sweep, &Control::default()).unwrap();
+        assert_eq!(found.kept, [true]);
+        found
+    };
+    let found = measure(drawing);
+    for index in by.iter().copied() {
+        let step = 1e-6;
+        let [low, high] = [-step, step].map(|step| {
+            let mut moved = drawing.to_vec();
+            moved[index] += step;
+            measure(&moved).values
+        });
+        for (metric, gradient) in found.gradients.iter().enumerate() {
+            let slope = (high[metric][0] - low[metric][0]) / (2.0 * step);
+            let off = (gradient[index] - slope).abs();
+            assert!(
+                off < 1e-7 * (1.0 + slope.abs()),
+                "{metric} {index}: {} {slope}",
+                gradient[index]
+            );
+        }
+    }
+}
+
+#[test]
+fn gradients_of_what_one_position_decides() {
+    let four_bar = Mechanism::new(&linkages::crank_rocker()).unwrap();
+    let joint = |name| four_bar.joint(name).unwrap();
+    let lines = [Line::Joints([joint("B"), joint("C")]), Line::Joints([joint("D"), joint("C")])];
+    let angle = LeastTransmission { lines, complement: false };
+    let (c, rocker) = (joint("C"), Coordinate::link(four_bar.link("rocker").unwrap()));
+    let height = Extreme::Greatest(Coordinate::joint(c, 1));
+    let quick = Extreme::Least(rocker.derivative(1));
+    let over = |metric| Part { metric, from: 1.0, to: 4.0, period: Some(TAU) };
+    let boxed = |metric: Span| Operand::Metric(Box::new(metric));
+    let quotient = Combination {
+        operation: Operation::Divide,
+        left: boxed(Span(Coordinate::joint(c, 0))),
+        right: boxed(Span(rocker)),
+    };
+    let part = over(Span(Coordinate::joint(c, 1)));
+    assert_gradients(&four_bar, &[&angle, &height, &quick, &part, &quotient]);
+
+    // The guide's own angle is a dimension.
+    let engine = Mechanism::new(&SliderCrank::description()).unwrap();
+    let guide = engine.dimensions().position("bore.angle").unwrap();
+    let ground = engine.link("ground").unwrap();
+    let rod = Line::Joints(["A", "B"].map(|name| engine.joint(name).unwrap()));
+    let lines = [rod, Line::Guide(ground, Some(guide))];
+    let pressure = LeastTransmission { lines, complement: true };
+    let negative = Combination {
+        operation: Operation::Multiply,
+        left: Operand::Number(-2.0),
+        right: Operand::Metric(Box::new(pressure)),
+    };
+    assert_gradients(&engine, &[&pressure, &negative]);
+}
+
 #[test]
 fn gradients_that_are_refused() {
     let mechanism = Mechanism::new(&SliderCrank::description()).unwrap();
     let bore = Coordinate::slide(mechanism.slide("bore").unwrap());
-    let (mean, span) = (Mean(bore), Span(bore));
+    let mean = Mean(bore);
     let q = turn(9);
     let refusal = |of: &[usize], by: &[usize]| {
         let sweep = Sweep {
-            metrics: &[&mean, &span],
+            metrics: &[&mean, &Moves],
             gradients: Gradients { of, by },
             ..Sweep::of(&mechanism, mechanism.drawing(), &q)
         };
         mechanism.measure(&sweep, &Control::default()).unwrap_err().to_string()
     };
-    assert!(refusal(&[1], &[0]).contains("metric 1 is not a mean"), "{}", refusal(&[1], &[0]));
-    assert!(refusal(&[2], &[0]).contains("metric 2 is not a mean"));
+    assert!(refusal(&[1], &[0]).contains("metric 1 has no gradient"), "{}", refusal(&[1], &[0]));
+    assert!(refusal(&[2], &[0]).contains("metric 2 has no gradient"));
     assert!(refusal(&[0], &[99]).contains("dimension 99"));
 }
 

@@ -95,7 +95,7 @@ impl<'m> MetricGradients<'m> {
                 .and_then(|&of| MetricGradient::new(mechanism, (metric, of), positions))
                 .ok_or_else(|| {
                     SolveError::Shape(format!(
-                        "metric {metric} has no gradient: it is no mean and knows no slopes"
+                        "metric {metric} has no gradient: it is not a mean and has no slopes"
                     ))
                 })
         });
