@@ -37,6 +37,7 @@ from assur.kinematics.result_columns import Buffers
 from assur.sweeps.terms import Metric
 
 __all__ = [
+    "Fit",
     "Flywheels",
     "Inverse",
     "KnownSigns",
@@ -327,14 +328,15 @@ class Run:
     def imbalance(self) -> tuple[float, float, float, float | None]: ...
 
 _Outcome: TypeAlias = Run | tuple[int, AssurError]
-_Outcomes: TypeAlias = tuple[list[_Float], list[_Float], list[str], npt.NDArray[np.uint8]]
 
 @final
 class Runs:
     def __new__(cls, states: list[_Outcome]) -> Self: ...
     def __reduce__(self) -> tuple[type[Runs], tuple[list[_Outcome]]]: ...
     def outcome(self, index: int) -> Run | AssurError: ...
-    def outcomes(self, drivers: int) -> _Outcomes: ...
+    def outcomes(
+        self, drivers: int
+    ) -> tuple[list[_Float], list[_Float], list[str], npt.NDArray[np.uint8]]: ...
     def at(self, indices: list[int], points: _Float, drivers: int) -> list[_Float]: ...
 
 @final
