@@ -8,10 +8,12 @@ import numpy as np
 
 import assur
 from assur import metric
-from support.browsers import chromium, wait_until
+from support.browsers import wait_until
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from playwright.sync_api import Browser
 
 
 # The crank from O to A as the page has it.
@@ -27,7 +29,7 @@ CURRENT = """() => {
 }"""
 
 
-def test_a_point_and_a_row_open_their_design(tmp_path: Path) -> None:
+def test_a_point_and_a_row_open_their_design(tmp_path: Path, browser: Browser) -> None:
     front = assur.pareto(
         assur.SliderCrank(0.1, 0.4),
         np.linspace(0.0, 2.0 * np.pi, 36, endpoint=False),
@@ -39,22 +41,22 @@ def test_a_point_and_a_row_open_their_design(tmp_path: Path) -> None:
     file = tmp_path / "front.html"
     front.to_html(file, degrees=True)
     complaints: list[str] = []
-    with chromium() as browser:
-        page = browser.new_page(viewport={"width": 1280, "height": 800})
-        page.on("console", lambda message: complaints.append(message.text))
-        page.on("pageerror", lambda error: complaints.append(str(error)))
-        page.on("requestfailed", lambda request: complaints.append(request.url))
-        page.goto(file.as_uri())
-        for index, what in ((0, None), (4, "svg a[href='#4'] circle"), (2, "td a[href='#2']")):
-            if what is not None:
-                page.click(f"nav {what}")
-            # The page is loaded anew: its context cannot be asked meanwhile.
-            page.wait_for_selector(f"main h1:text-is('design {index}')")
-            # Numbers of a page are float32.
-            crank = page.evaluate(CRANK)
-            assert abs(crank - front[index].dimensions["crank.length"]) < 1e-6
-            # The point and the row.
-            assert page.evaluate(CURRENT) == [f"#{index}"] * 2
-        page.keyboard.press("Space")
-        wait_until(page, "assurPage.player.isPlaying", complaints)
+    page = browser.new_page(viewport={"width": 1280, "height": 800})
+    page.on("console", lambda message: complaints.append(message.text))
+    page.on("pageerror", lambda error: complaints.append(str(error)))
+    page.on("requestfailed", lambda request: complaints.append(request.url))
+    page.goto(file.as_uri())
+    for index, what in ((0, None), (4, "svg a[href='#4'] circle"), (2, "td a[href='#2']")):
+        if what is not None:
+            page.click(f"nav {what}")
+        # The page is loaded anew: its context cannot be asked meanwhile.
+        page.wait_for_selector(f"main h1:text-is('design {index}')")
+        # Numbers of a page are float32.
+        crank = page.evaluate(CRANK)
+        assert abs(crank - front[index].dimensions["crank.length"]) < 1e-6
+        # The point and the row.
+        assert page.evaluate(CURRENT) == [f"#{index}"] * 2
+    page.keyboard.press("Space")
+    wait_until(page, "assurPage.player.isPlaying", complaints)
+    page.close()
     assert complaints == []
