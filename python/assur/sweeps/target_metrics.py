@@ -58,7 +58,7 @@ def path_error(
     polyline through the target points: the Chamfer distance. Means are by length: of T over the
     middles of 256 equal parts, of C over its corners, each for half of both segments there.
 
-    ``"ordered"``: √(mean of |T(s) − C(s)|²) / R at the middles of 256 equal parts s of both
+    ``"ordered"``: ``√(mean of |T(s) − C(s)|²) / R`` at the middles of 256 equal parts s of both
     lengths, in the better direction; of a closed target from its best start. For an open target
     the path goes from the first position to the last. 2π times its square is the ordered distance
     (OD) by which learned methods are compared.
@@ -193,7 +193,7 @@ def function_error(
 def pose_error(link: str, poses: npt.ArrayLike, *, length: float | None = None) -> Metric:
     """How far a link passes from poses that it is to take.
 
-    √(Σ Dᵢ² / N) with Dᵢ the least √(|Δp|² / ℓ² + Δφ²) along the motion: Δp from pose i to the
+    √(Σ Dᵢ² / N) with Dᵢ the least ``√(|Δp|² / ℓ² + Δφ²)`` along the motion: Δp from pose i to the
     origin of the link's frame, Δφ to its angle (within half a turn). Between positions both change
     in proportion; from the last position to the first where q goes once round in even steps,
     without its end, and the link is then where it was.
