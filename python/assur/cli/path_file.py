@@ -64,8 +64,7 @@ def _numbers(path: str, line: int, row: list[str], columns: list[int], what: str
     numbers = [float(word) for word in words if _is_number(word)]
     if len(numbers) < len(columns) or not all(map(math.isfinite, numbers)):
         needed = {2: "two", 3: "three"}[len(columns)]
-        message = (
-            f"{path}, line {line}: {' '.join(row)[:80]!r} is no {what}: {needed} numbers are needed"
-        )
+        shown = repr(" ".join(row)[:80])
+        message = f"{path}, line {line}: {shown} is not a {what}: {needed} numbers are needed"
         raise InputError(message)
     return numbers

@@ -116,7 +116,7 @@ def _measured(one: Found, asked: Asked, spent: tuple[float, int]) -> DesignFit |
         q=next(iter(positions.values()), np.zeros(0)),
         positions=positions,
         full_rotation=asked.full_rotation or bool(mechanism.limits().full_rotation),
-        transmission_angle=least_apex(mechanism, travel)[0],
+        transmission_angle=least_apex(mechanism, travel)[0] if mechanism.assembly else np.nan,
         sensitivity=max(sensitivities.values(), default=error),
         sensitivities=sensitivities,
         placement=tuple(free[-4:]) if freedom == "similarity" else None,

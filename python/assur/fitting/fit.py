@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
     from assur.fitting.design import DesignFit
     from assur.fitting.effort import Effort, Progress
+    from assur.fitting.goals import Goal
     from assur.kinematics.mechanism import Mechanism
     from assur.sweeps.terms import Condition
 
@@ -154,12 +155,26 @@ def fit(
     if mechanism.driver_count != 1:
         message = f"mechanism has {mechanism.driver_count} drivers: fit is for one"
         raise InputError(message)
+    if any(mechanism.core.redundant):
+        names = ", ".join(repr(one) for of in mechanism.core.redundant for one in of)
+        message = f"{names} is redundant: changing one dimension alone would break its fit"
+        raise InputError(message)
     goals, metrics = checked_goals(mechanism, targets, timing, closed, similarity)
     size = max([goal.radius for goal in goals if goal.in_radii], default=drawn_size(mechanism))
     variables = checked_variables(mechanism, vary, bounds, ties, size)
     limits, must_turn = checked_limits(mechanism, where)
     goes_round = any(goal.goes_round for goal in goals) or not goals
+    is_slide = isinstance(mechanism.driver, str) and mechanism.driver in mechanism.slides
+    if is_slide:
+        _refuse_for_slides(goals, mechanism.driver, full_rotation)
+        goes_round = False
     turns = goes_round if full_rotation is None else flag(full_rotation, "full_rotation")
+    if not (goals or turns or must_turn):
+        message = (
+            "full_rotation=False: metrics alone are measured over a whole turn; leave it out, or "
+            "add a path, a function or poses"
+        )
+        raise InputError(message)
     asked = Asked(
         mechanism=mechanism,
         goals=goals,
@@ -231,6 +246,23 @@ class Course:
         effort = checked_effort(time_limit, evaluations, self.core.evaluations)
         with reporter(progress) as report:
             return self.run(effort, report)
+
+
+def _refuse_for_slides(goals: list[Goal], driver: Any, full_rotation: Any) -> None:
+    """Refuse what a slide cannot do as a driver: turn, or be sought over a turn."""
+    if full_rotation:
+        message = f"full_rotation: the driver {driver!r} is a slide, which does not turn"
+        raise InputError(message)
+    for goal in goals:
+        if goal.parts[2] in ("ordered", "free"):
+            message = (
+                f"targets[{goal.name!r}]: the driver {driver!r} is a slide: say by timing= which "
+                "value it has at each position, or drive a link"
+            )
+            raise InputError(message)
+    if not goals:
+        message = f"targets: metrics alone need a driver that turns, and {driver!r} is a slide"
+        raise InputError(message)
 
 
 def _assemblies(m: Mechanism) -> list[list[tuple[str, int]]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -18,6 +19,11 @@ __all__ = ["Fit"]
 
 # Lengths that a report names as the most sensitive.
 NAMED = 3
+
+
+def angle_cell(angle: float) -> str:
+    """Return an angle as texts show it; a dash for none."""
+    return "–" if math.isnan(angle) else shown(angle, "°")
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -39,7 +45,7 @@ class Fit:
         Whether the driver goes round, by ``mechanism.limits()``.
     transmission_angle : float
         The least transmission angle of a dyad over the travel, rad: over the whole turn, or from
-        the first position to the last.
+        the first position to the last; NaN of a mechanism without dyads.
     sensitivity : float
         The greatest error after one length has changed by ±1e-3 of itself; infinite if the
         mechanism then does not move as it must.
@@ -99,7 +105,7 @@ class Fit:
         lines = [
             self._first_line(),
             *(condition.line() for condition in self._conditions),
-            f"{'least transmission':<22} {shown(self.transmission_angle, '°')}",
+            f"{'least transmission':<22} {angle_cell(self.transmission_angle)}",
             f"{'full turn':<22} {turn}",
             f"{'lengths ±0.1 % each':<22} error at most {self.sensitivity:.3g}: {sensitive}",
             f"{'found in':<22} {effort}, seed {self.seed}",
@@ -124,7 +130,7 @@ class Fit:
         """
         return {
             "error": f"{self.error:.4g}",
-            "transmission": shown(self.transmission_angle, "°"),
+            "transmission": angle_cell(self.transmission_angle),
             "full turn": "yes" if self.full_rotation else "no",
             "±0.1 %": f"{self.sensitivity:.3g}",
         }

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.kinematics.mechanism import Mechanism
 
+# Sizes of which squares are numbers, m.
+LEAST_SIZE, MOST_SIZE = 1e-60, 1e60
 # Kind, name, component, weight, what it is to be, whether whole turns do not matter.
 Number: TypeAlias = tuple[str, str, int, float, list[float], bool]
 # Numbers, weights, timing, coordinates, whether it is closed, what is free.
@@ -40,7 +42,7 @@ class Goal:
     radius : float
         Root mean square of what is wanted, from its mean: m, or rad of a function of an angle.
     in_radii : bool
-        Whether its error is told over that.
+        Whether its error is over that.
     goes_round : bool
         Whether the driver is to turn fully unless the user says otherwise.
     """
@@ -80,7 +82,22 @@ def checked_goals(
             goals.append(
                 _poses(m, name, known if timing is None else replace(known, timing=timing))
             )
+    _refuse_unused(goals, timing, closed, similarity)
     return goals, metrics
+
+
+def _refuse_unused(goals: list[Goal], timing: Any, closed: Any, similarity: Any) -> None:
+    """Refuse options of paths and poses where there are none."""
+    kinds = {goal.parts[0][0][0] for goal in goals if goal.in_radii}
+    for option, is_given, of in (
+        ("timing", timing is not None, {"joint", "origin"}),
+        ("closed", closed is not None, {"joint"}),
+        ("similarity", similarity is not False, {"joint"}),
+    ):
+        if is_given and not kinds & of:
+            what = "paths or poses" if "origin" in of else "paths"
+            message = f"{option} is for {what}, and no target is one: leave it out"
+            raise InputError(message)
 
 
 def _known(m: Mechanism, name: str, target: Any) -> Path | Function | Poses:
@@ -219,6 +236,13 @@ def _finite(rows: Float, what: str) -> None:
 
 def _radius(points: Float, what: str) -> float:
     """Return the root mean square distance of points from their centroid."""
+    with np.errstate(over="ignore"):
+        extent = float(np.ptp(points, axis=0).max())
+    if extent > 0.0 and not LEAST_SIZE < extent < MOST_SIZE:
+        message = (
+            f"{what} is {extent:g} m long or high: from {LEAST_SIZE:g} to {MOST_SIZE:g} m is needed"
+        )
+        raise InputError(message, value=extent)
     radius = float(np.sqrt(((points - points.mean(axis=0)) ** 2).sum(axis=1).mean()))
     if not radius > 0.0:
         message = f"{what}: all points are {short(tuple(points[0].tolist()))}: they must differ"
@@ -229,11 +253,17 @@ def _radius(points: Float, what: str) -> float:
 def _weights(weights: Any, weight: Any, count: int, what: str) -> list[float]:
     """Return the square roots' weights: residuals count so many times."""
     whole = not_negative(weight, f"{what}: weight")
+    if whole == 0.0:
+        message = f"{what}: weight is 0: leave the target out"
+        raise InputError(message)
     if weights is None:
         return [whole] * count
     each = np.atleast_1d(real_array(weights, f"{what}: weights"))
     if each.shape != (count,) or not (each >= 0.0).all():
         message = f"{what}: weights has the shape {each.shape}; {count} numbers from 0 are needed"
+        raise InputError(message)
+    if not each.any():
+        message = f"{what}: all {count} weights are 0: one at least must be more"
         raise InputError(message)
     return [float(whole * one) for one in each]
 

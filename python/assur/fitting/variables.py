@@ -84,7 +84,9 @@ def matching_names(known: list[str], patterns: Any, what: str, default: str) -> 
     for pattern in checked_names(default if patterns is None else patterns, what):
         matching = [name for name in known if fnmatchcase(name, pattern)]
         if not matching:
-            message = f"{what}: {pattern!r} is no dimension, nor a pattern of some: {short(known)}"
+            message = (
+                f"{what}: {pattern!r} is not a dimension, nor a pattern of any: {short(known)}"
+            )
             raise InputError(message)
         chosen += [name for name in matching if name not in chosen]
     return chosen

@@ -84,7 +84,7 @@ def test_words_that_are_wrong() -> None:
     assert "NAME=FROM:TO" in refused(
         *SOURCE, "--path", file, "--bounds", "coupler.length=3", code=2
     )
-    assert "is no dimension" in refused(*SOURCE, "--path", file, "--vary", "rod.length")
+    assert "is not a dimension" in refused(*SOURCE, "--path", file, "--vary", "rod.length")
     assert "there is no 'Q'" in refused(*SOURCE, "--path", file, "--of", "Q")
     assert "three numbers are needed" in refused(*SOURCE, "--path", file, "--timing")
     assert "not a condition" in refused(*SOURCE, "--path", file, "--where", "span(P.x)")

@@ -259,10 +259,10 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     "equal points": ({"targets": {"P": [(1.0, 2.0)] * 3}}, "they must differ"),
     "NaN": ({"targets": {"P": [(1.0, 2.0), (np.nan, 1.0)]}}, "row 1 of 2"),
     "timing": ({"timing": [1.0, 2.0]}, "24 finite coordinates"),
-    "vary": ({"vary": ["rod.length"]}, "'rod.length' is no dimension"),
+    "vary": ({"vary": ["rod.length"]}, "'rod.length' is not a dimension"),
     "bounds order": ({"bounds": {"crank.length": (2.0, 1.0)}}, "the least comes first"),
     "bounds sign": ({"bounds": {"crank.length": (-2.0, -1.0)}}, "must be positive"),
-    "bounds name": ({"bounds": {"krank.length": (1.0, 2.0)}}, "is no dimension"),
+    "bounds name": ({"bounds": {"krank.length": (1.0, 2.0)}}, "is not a dimension"),
     "tie": ({"ties": [("crank.length",)]}, "'follower', 'leader'"),
     "tie twice": (
         {"ties": [("crank.length", "rocker.length"), ("crank.length", "coupler.length")]},
@@ -271,6 +271,25 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     "where": ({"where": [0.7]}, "a condition on a metric"),
     "no gradient": ({"where": [metric.time_ratio("rocker") > 1.2]}, "has no gradient"),
     "seed": ({"seed": -1}, "seed"),
+    "no weight": ({"targets": {"P": target.Path(path(), weight=0.0)}}, "weight is 0"),
+    "no weights": (
+        {"targets": {"P": target.Path(path(), weights=np.zeros(24))}},
+        "all 24 weights are 0",
+    ),
+    "too large": ({"targets": {"P": path() * 1e100}}, r"e\+100 m long"),
+    "too small": ({"targets": {"P": path() * 1e-100}}, "e-100 m long"),
+    "similarity of a function": (
+        {"targets": {"rocker": ([0.1, 0.4], [1.0, 1.1])}, "similarity": True},
+        "similarity is for paths",
+    ),
+    "timing of a function": (
+        {"targets": {"rocker": ([0.1, 0.4], [1.0, 1.1])}, "timing": [0.1, 0.4]},
+        "timing is for paths or poses",
+    ),
+    "metrics over a part": (
+        {"targets": {"s": target.Near(metric.span("rocker"), 1.0)}, "full_rotation": False},
+        "over a whole turn",
+    ),
     "robust": ({"robust": 2.0}, "robust"),
     "time": ({"time_limit": 0.0}, "time_limit"),
 }
@@ -282,6 +301,29 @@ def test_what_is_refused(which: str) -> None:
     arguments: dict[str, Any] = {"targets": {"P": path()}, "evaluations": 1, **options}
     with pytest.raises(assur.InputError, match=text):
         assur.fit(four_bar(), arguments.pop("targets"), **arguments)
+
+
+def test_machines_that_are_refused() -> None:
+    with pytest.raises(assur.InputError, match="is redundant"):
+        assur.fit(assur.examples.locomotive(), {"P": path()})
+    ram = assur.SliderCrank(0.05, 0.2).with_driver("bore", q=1.0)
+    with pytest.raises(assur.InputError, match="'bore' is a slide: say by timing="):
+        assur.fit(ram, {"A": path()})
+    with pytest.raises(assur.InputError, match="which does not turn"):
+        assur.fit(ram, {"crank": ([0.2, 0.22], [0.9, 0.7])}, full_rotation=True)
+    with pytest.raises(assur.InputError, match="metrics alone"):
+        assur.fit(ram, {"s": target.Near(metric.span("crank"), 1.0)})
+    wanted = ([0.2, 0.22, 0.24], [0.9, 0.7, 0.4])
+    assert assur.fit(ram, {"crank": wanted}, evaluations=1)[0].error < 1e-3
+
+
+def test_without_dyads_there_is_no_transmission_angle() -> None:
+    k = np.arange(1, 11)
+    m = assur.ClassIV(joints={str(n): (np.cos(n), np.sin(2 * n)) for n in k})
+    points = [(0.0, 0.0), (0.5, 0.4), (1.0, 0.5)]
+    fit = assur.fit(m, {"4": points}, evaluations=1)[0]
+    assert np.isnan(fit.transmission_angle)
+    assert fit.cells()["transmission"] == "–"
 
 
 def test_impossible_goals_say_what_is_missed() -> None:

@@ -263,7 +263,7 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     "no joint": ({"minimize": {"x": metric.span("K.x")}}, "K"),
     "no bounds": ({"bounds": {}}, "a population is spread over them"),
     "bounds": ({"bounds": {"rod.length": (2.0, 1.0)}}, "the least comes first"),
-    "unknown": ({"bounds": {"rot.length": (1.0, 2.0)}}, "'rot.length' is no dimension"),
+    "unknown": ({"bounds": {"rot.length": (1.0, 2.0)}}, "'rot.length' is not a dimension"),
     "unbounded": ({"vary": "*"}, "bounds: 'ground.O.x' varies and has none"),
     "a tie": ({"ties": [("rod.length", "bore.offset")]}, "which does not vary"),
     "no ties": ({"ties": 0.5}, "ties is 0.5: a list"),

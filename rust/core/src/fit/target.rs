@@ -107,7 +107,7 @@ impl FitTarget {
         self.numbers.iter().map(of).sum()
     }
 
-    /// The points of a path; `None` if it is no path.
+    /// The points of a path; `None` if it is something else.
     pub(super) fn points(&self) -> Option<Vec<[f64; 2]>> {
         let [x, y, ..] = self.numbers.as_slice() else { return None };
         let is_point = matches!(x.quantity, Quantity::Joint(_) | Quantity::Origin(_))

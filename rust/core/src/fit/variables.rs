@@ -75,7 +75,7 @@ impl Variables {
         }
     }
 
-    /// The values of the variables that give these dimensions; `None` if there are none.
+    /// The values of the variables that give these dimensions; `None` if no values do.
     pub(super) fn values(&self, dimensions: &[f64]) -> Option<Vec<f64>> {
         let value = |one: &Variable| {
             let &(dimension, rate) = one.moves.first()?;
